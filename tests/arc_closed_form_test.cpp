@@ -314,7 +314,7 @@ TEST(ArcClosedForm, RoundedStarsAreTruncated) {
       branches_early |= node.kind != NodeKind::leaf && node.disk.radius < 1.01 * radius;
     if (branches_early) continue;
     EXPECT_EQ(certificate.curvature_leaves, n);
-    // What is cut off a corner of the angle a is radius / sin(a / 2) long.
+    // The length cut off at a corner of the angle a is radius / sin(a / 2).
     double length = total_length(*sharp);
     for (std::size_t i = 0; i < n; ++i) {
       const Vec2 d = polygon.points[(i + 1) % n] - polygon.points[i];

@@ -235,7 +235,7 @@ TEST(RandomSplines, AreVerifiedAndKeepTheirApices) {
         fine_error = report.largest_error;
       }
       EXPECT_EQ(now, *apices);
-      // What is within a distance of the curve changes no distance to it by more.
+      // Points within this distance of the curve change no distance to it by more.
       EXPECT_NEAR(radius, deepest, report.largest_error + fine_error + 1e-14);
     }
   }

@@ -82,7 +82,7 @@ bool inside_even_odd(const Rings& rings, Vec2 p) {
   return inside;
 }
 
-/// What build_shape() promises, and the even-odd rule beside each edge.
+/// Checks the guarantees of build_shape(), and the even-odd rule next to each edge.
 void expect_contract(const Rings& rings, const Shape& shape) {
   const double size = diagonal(bounding_box(shape));
   ASSERT_TRUE(shape.bulges.empty() || shape.bulges.size() == shape.points.size());
@@ -352,7 +352,7 @@ TEST(ArcContacts, TangentCirclesTouch) {
   }
 }
 
-/// Three petals that meet in one point: what is left between them there has no area.
+/// Three petals that meet in one point: the region between them there has no area.
 TEST(ArcContacts, HolesWithoutAreaAreDropped) {
   const Shape shape = built({{{{7.1128056983011049e-15, 2.0374722137188794e-14},
                                {1.0000000000000071, -0.14999999999998614},
@@ -847,7 +847,7 @@ TEST(ArcShape, SideBesideItsOwnChordByLessThanAnApexRounds) {
   }
 }
 
-/// Where edges all but touch, what is merged does not depend on how the rings lie.
+/// If edges almost touch, the result of merging does not depend on the orientation of the rings.
 TEST(ArcShape, OfEdgesThatAllButTouchIsThatOfItsImages) {
   constexpr double x = 5.941298916885756e+70, y = 5.941298916885756e+57;
   const std::array<Ring, 3> rings{

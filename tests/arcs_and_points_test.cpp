@@ -124,7 +124,7 @@ const std::vector<NamedGraph> graphs{
       point(6.92196148754676e-15, 1.2540938804692499e-14)}},
     // One disk touches two points within the tolerance, but the disks between them lie elsewhere.
     {"TwoPointsInOnePlace", {{{{0, -1}, {0, 1}}, {1}}, point(-2.2e-16, 0), point(-1e-14, 1e-15)}},
-    // A node in a point's circle stands for both sides of the ellipse around another point.
+    // A node in a point's circle represents both sides of the ellipse around another point.
     {"ANodeOnBothSidesOfAnEllipse",
      {{{{0.78021111837634183, 0.73021349911136313}, {-0.78021111837634194, -0.73021349911136302}},
        {1, 1},

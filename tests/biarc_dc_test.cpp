@@ -89,7 +89,7 @@ std::vector<std::string> compare(const Shape& shape, std::uint64_t seed, double 
   if (!certificate.passed && failures.empty()) failures.push_back("not passed, without a reason");
   const auto other = compute(shape, options_for(method::Disks{}));
   if (!other) return {"disks: not computed: " + to_string(other.error())};
-  // What the other method has wrong cannot be compared with.
+  // Errors of the other method leave nothing to compare with.
   if (!verify(shape, *other, {.threads = 1}).passed) return failures;
   const double size = diagonal(bounding_box(shape));
   const Invariants own = invariants_of(*axis, size), theirs = invariants_of(*other, size);

@@ -151,7 +151,7 @@ std::vector<Place> places_of(const Graph& graph, double together) {
   return places;
 }
 
-/// For every place of one graph, one of the other; returns what is missing, in words.
+/// Finds for every place of one graph a place of the other; returns a text about missing ones.
 std::string missing(const std::vector<Place>& from, const std::vector<Place>& in, double near) {
   std::vector<bool> used(in.size(), false);
   for (const Place& place : from) {
@@ -276,7 +276,7 @@ std::optional<std::vector<SeparatingEdge>> edges_of_boost(const PlanarGraph& pla
   return form.edges();
 }
 
-/// What one graph has and the other has not, in words; nothing where Boost errs.
+/// A text about an edge that only one graph has, empty if there is none; none if Boost is wrong.
 std::optional<std::string> compare_planar_graphs(const PlanarGraph& planar_graph) {
   const Box frame = enclosure_around(planar_graph);
   const auto diagram = voronoi_diagram(planar_graph, {.threads = 1}, frame);

@@ -193,13 +193,13 @@ TEST(Buffer, MovesWithThePlanarGraph) {
       ASSERT_TRUE(planar_graph.ok());
       const auto offsets =
           offset_curves(*planar_graph, std::vector{scale * distances[0], scale * distances[1]});
-      // What is near to each other is no longer distinct far away.
+      // Points close to each other may coincide far from the origin.
       if (!offsets && offsets.error().code == ErrorCode::unsupported && symmetry.dx == 1e7)
         continue;
       ASSERT_TRUE(offsets.ok()) << to_string(offsets.error());
       const test::Measures moved = test::measures_of(*offsets, scale);
       ASSERT_EQ(expected.rings, moved.rings);
-      // What a shift far away rounds off.
+      // The rounding error of a shift far from the origin.
       const double slack = 1e-9 + 1e-13 * std::abs(symmetry.dx) / scale;
       for (std::size_t i = 0; i < moved.areas.size(); ++i) {
         EXPECT_NEAR(expected.areas[i], moved.areas[i], slack * (size + 1));
@@ -270,7 +270,7 @@ Sum sum_of(const Offsets& offsets, double clearance) {
   return sum;
 }
 
-/// Before it grows lines, GEOS takes away of them what is smaller than a hundredth of the distance.
+/// Before GEOS buffers lines, it removes details smaller than a hundredth of the distance.
 double simplified(const Offsets& offsets, double distance) {
   double around = 0;
   for (const OffsetRegion& region : offsets.regions) around += length(region);

@@ -172,7 +172,7 @@ TEST(Carve, ChordsOfRoundWallsDoNotGouge) {
          {CarveOptions{.angle = 90, .depth = 1}, CarveOptions{.angle = 0, .depth = 1, .tool = 2}}) {
       const Carving carving = carving_of(shape, options);
       EXPECT_LE(gouge_of(shape, carving, chord), 1e-12) << chord;
-      // And within the chord of the arcs: what is cut is as wide as that, less the chord.
+      // With chords for arcs, the cut is narrower by up to their distance.
       const test::Cutter cutter{carving.tip_radius, carving.slope};
       Carving chords = carving;
       for (ToolPath& path : chords.paths) path.points = without_arcs(path, chord);
@@ -592,7 +592,7 @@ TEST(Carve, NeitherGougesNorLeavesAnything) {
                              ? options.depth
                              : std::min(carving->deepest, (options.tool / 2 - tip) / slope +
                                                               (options.tool > 0 ? 0.0 : 1e300));
-    // What may remain: see carve().
+    // The material that may remain: see carve().
     const double left = slope > 0 ? (3 * options.chord + (tip > 0 ? 0 : carving->step)) / slope : 0;
     EXPECT_LE(gouge_of(shape, *carving, 1e-6 * (tip + slope * carving->deepest)), 1e-6 * deepest);
     for (int i = 0; i < 60; ++i) {

@@ -443,7 +443,7 @@ TEST(ClearancePart, EndsWhereTheDiskJustFits) {
       for (const Edge& edge : part.edges)
         for (const double t : {0.0, 0.3, 0.6, 1.0})
           ASSERT_GE(disk_at(part, edge, t).radius, clearance - 1e-9 * deepest);
-      // What is missing is narrower.
+      // The missing part is narrower.
       double wide = 0;
       for (const Edge& edge : axis.edges)
         for (int i = 0; i < 100; ++i)

@@ -1,4 +1,4 @@
-// Partial collapse: closed forms, and what holds for random shapes.
+// Partial collapse: closed forms, and properties that hold for random shapes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What compute() promises about its options.
+// The guarantees of compute() about its options.
 
 #include "medial/compute.h"
 

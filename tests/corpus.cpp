@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a whole file holds, and how many of its features its README calls invalid.
+/// The results for a whole file, and the number of its features that its README calls invalid.
 struct File {
   fs::path path;
   std::vector<Case> cases;
@@ -43,7 +43,7 @@ struct File {
 struct Row {
   std::size_t verified = 0, refused = 0, failed = 0;
   std::map<std::string, std::size_t> codes;
-  std::vector<std::string> remarks;  ///< what must not be
+  std::vector<std::string> remarks;  ///< failures
 };
 
 /// The invalid features of each file that a README speaks of, by path below its folder.

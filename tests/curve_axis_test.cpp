@@ -219,7 +219,7 @@ std::vector<CurvatureError> curvature_errors(const Contour& contour) {
     }
     const std::vector<AxisJet> jets = jets_along(one, branch);
     EXPECT_EQ(jets.size() + 2, points.size());
-    // What moving the disks by 1e-13 changes, over what they are off by.
+    // Moves the disks by 1e-13, a thousand times their error.
     constexpr double moved = 1e-13, off = 1e-16;
     for (Node& node : one.nodes) {
       node.disk.center.x += random.between(-moved, moved);
@@ -357,7 +357,7 @@ MedialAxis graph_of(std::size_t nodes, const std::vector<std::array<std::uint32_
   return axis;
 }
 
-/// What has a cycle too many or too few, or is in two parts, is refused.
+/// An axis that has a cycle too many or too few, or two parts, is refused.
 TEST(CurveAxis, AnAxisHasACycleForEachHole) {
   const auto is_right = [](const MedialAxis& axis, std::size_t holes) {
     const Status status = curve_axis::check_cycles(axis, holes);
@@ -469,7 +469,7 @@ TEST(CurveAxis, RefusalsNameAFitThatWouldDo) {
   EXPECT_TRUE(followed.ok()) << followed.error().text;
 }
 
-/// A fit that goes astray names another fit of what was there before, not of itself.
+/// If the method fails on a fit, the error suggests another fit of the original, not of the fit.
 TEST(CurveAxis, RefusedFitsNameAFitOfTheSameOutline) {
   const std::vector<Vec2> outer{{0, 0}, {10, 0}, {10, 8}, {0, 8}};
   const std::vector<Vec2> hole{{3, 3}, {6, 3.5}, {5, 6}, {3.2, 5}};

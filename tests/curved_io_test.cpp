@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What needs DXF: skipped where medial::io is built without.
+/// Tests that need DXF: skipped if medial::io is built without it.
 class CurvedDxf : public CurvedIo {
  protected:
   void SetUp() override {
@@ -108,7 +108,7 @@ TEST_F(CurvedDxf, BlocksAndMirrors) {
                    "0 INSERT\n8 D\n2 missing\n10 0\n20 0\n",
                    block));
   ASSERT_EQ(data.items.size(), 3U);
-  // What stands in the drawing itself comes before what is inserted.
+  // Entities of the drawing itself come before inserted ones.
   expect_circle(data.items[0].contours[0], {-5, 0}, 1, false);
   ASSERT_EQ(data.items[1].contours.size(), 2U);
   expect_circle(data.items[1].contours[0], {10, 0}, 2, true);
@@ -266,7 +266,7 @@ TEST_F(CurvedIo, FontOutlines) {
   EXPECT_EQ(data->items[1].attributes[1].second, "2");
   EXPECT_EQ(data->items[0].contours[0].role, RingRole::winding);
   EXPECT_FALSE(data->y_down);
-  // Advances place what follows to the right.
+  // Advances place the following glyphs to the right.
   const auto left = [](const Feature& feature) {
     double x = std::numeric_limits<double>::infinity();
     for (const Contour& contour : feature.contours) {

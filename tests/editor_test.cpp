@@ -82,7 +82,7 @@ Count edit_shapes(EditKinds kinds, std::uint64_t seeds) {
     const auto shape = build_shape(shape_to_edit(seed, kinds));
     if (!shape || shape->points.size() > largest) continue;
     auto editor = Editor::make(*shape);
-    if (!editor) continue;  // what compute() refuses
+    if (!editor) continue;  // compute() refuses the shape
     Mirror mirror(*editor);
     Edits edits(seed, kinds);
     auto vertices = static_cast<std::uint32_t>(shape->points.size());
@@ -150,7 +150,7 @@ TEST(Editor, InsertsMovesAndRemovesAHole) {
   Editor editor = editor_of(rectangle(200, 10));
   const std::size_t before = editor.axis().edges.size();
   const Ring square{{{60, 4}, {62, 4}, {62, 6}, {60, 6}, {60, 4}}, RingRole::any, {}};
-  // The whole axis of a rectangle is about as large as what changes; with teeth it is not.
+  // The changed part of a rectangle's axis is about the whole axis; with teeth it is not.
   for (int i = 0; i < 40; ++i)
     ASSERT_TRUE(
         editor.insert(vertex_at(editor, {0, 0}), {197 - 4.75 * i, 0.5 * (i % 2) - 0.25}).ok());
@@ -265,7 +265,7 @@ TEST(Editor, KeepsAHoleInItsOuterCircle) {
   EXPECT_EQ(fault_of(editor), "");
 }
 
-/// A circle has one node, in its centre; what it touches is as near to that as its own arcs.
+/// A circle has one node, in its centre; its distance to the touched sites is as exact as its arcs.
 TEST(Editor, KnowsWhichComponentACircleIs) {
   for (int i = 1; i < 16; ++i) {
     const double radius = i, width = 50 + i;

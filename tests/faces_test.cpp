@@ -1,4 +1,4 @@
-// What the bindings of Python and JavaScript share.
+// The parts that the bindings of Python and JavaScript share.
 #include <gtest/gtest.h>
 
 #include <any>

@@ -44,7 +44,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// What a thread is at, for the watchdog and for the signal handler.
+/// The current task of a thread, for the watchdog and for the signal handler.
 struct Work {
   std::atomic<std::uint64_t> seed = 0;
   std::atomic<bool> file = false;     ///< at the seed's file, not at its shape
@@ -316,7 +316,7 @@ std::optional<std::string> fault_of_pack(const std::string& path) {
   return std::nullopt;
 }
 
-/// What is wrong about how a file is taken, if anything.
+/// A text about what is wrong with reading a file, or none.
 std::optional<std::string> fault_of_file(const std::string& path) {
   if (path.ends_with(".mpk")) return fault_of_pack(path);
   const auto dataset = io::read_document(path);

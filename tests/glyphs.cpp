@@ -38,7 +38,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is slower than this is a failure of its own.
+/// A slower glyph is a failure of its own.
 constexpr double longest_seconds = 10;
 
 struct Settings {
@@ -180,7 +180,7 @@ std::vector<Vec2> drawn_corners(const Shape& shape) {
   return corners;
 }
 
-/// Compares the ends of radius 0 with the corners. What cannot be computed counts for nothing.
+/// Compares the ends of radius 0 with the corners. Leaves out glyphs that cannot be computed.
 void compare_ends(Feature feature, Ends& ends) {
   Document<Feature> one;
   one.items.push_back(std::move(feature));

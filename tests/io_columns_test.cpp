@@ -73,7 +73,7 @@ TEST_F(Columns, LoseNothing) {
   EXPECT_EQ(features->items[0].rings[0].points, file.items[0].shape.points);
 }
 
-/// As the format asks: what any program for it reads.
+/// Reads the file by the format's definition, as any other program would.
 TEST_F(Columns, FollowEachOtherWithoutGaps) {
   ASSERT_TRUE(write_axes(path("a.safetensors"), "", two_items()).ok());
   const std::string file = content("a.safetensors");

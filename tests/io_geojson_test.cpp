@@ -108,7 +108,7 @@ TEST_F(Geojson, LongNumbersAreTheNearestDoubles) {
   }
 }
 
-// What the reader leaves to GDAL, or would not read alike.
+// Input that the reader passes on to GDAL, since the two might read it differently.
 TEST_F(Geojson, ThatIsUnusualIsThatOfGdal) {
   for (const char* properties :
        {R"({"d":"2020-01-31"})", R"({"t":"12:30"})", R"({"o":{"a":1}})", R"({"l":[1,2]})",
@@ -316,7 +316,7 @@ class OddCollections {
   std::size_t number_kinds_ = 0;
 };
 
-// GDAL reads by its own lax rules: what this reader takes, it has to understand as GDAL does.
+// GDAL has laxer rules: input that this reader accepts must have the same meaning for GDAL.
 TEST_F(Geojson, OddFilesAreThoseOfGdal) {
   const auto count = static_cast<int>(test::number_from("MEDIAL_PROPERTY_COUNT", 1000));
   OddCollections collections(7);

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 using MeshFiles = test::ScratchFolder;
 
-/// What this build reads.
+/// The formats that this build reads.
 #ifdef MEDIAL_MESH
 const std::vector<std::string> formats = {"obj", "stl", "ply", "off"};
 #else
@@ -246,7 +246,7 @@ TEST_F(MeshFiles, ThatAreDamagedAreReadOrRefused) {
   }
   EXPECT_GT(refused, 1000);
   EXPECT_GT(read, 10);
-  // What counts too much takes no memory.
+  // A file that claims too many elements takes no memory.
   std::string large = text_of(mesh, "ply");
   large.replace(large.find("face 12"), 7, "face 2000000000");
   EXPECT_EQ(io::read_mesh(write("large.ply", large)).error().code, ErrorCode::malformed);
@@ -320,7 +320,7 @@ TEST_F(MeshFiles, HoldTheSurface) {
     const Status written = io::write_voxels(path("axis." + format), "", *axis, *solid, 300);
     ASSERT_TRUE(written.ok()) << to_string(written.error());
   }
-  // What is written as triangles is read as such.
+  // Files written as triangles are read as triangles.
   const auto read = io::read_mesh(path("axis.ply"));
   ASSERT_TRUE(read.ok()) << to_string(read.error());
   EXPECT_EQ(read->vertices, surface.vertices);

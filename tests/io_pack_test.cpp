@@ -108,7 +108,7 @@ TEST(PackFiles, AreNoBombs) {
   ASSERT_FALSE(file.ok());
   EXPECT_TRUE(file.error().code == ErrorCode::too_large ||
               file.error().code == ErrorCode::malformed);
-  // What compresses beyond all measure is stored as it is, and comes back.
+  // Data that would compress too well is stored uncompressed, and is restored.
   io::PackFile large;
   large.code[1].assign(50'000'000, 0);
   const auto packed = io::pack_bytes(large);

@@ -1,4 +1,4 @@
-// Axes that are written while they grow: what write_axes() writes, in another order.
+// Axes that are written while they grow: the same content as by write_axes(), in another order.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ class InParts : public test::ScratchFolder {
     return compute_axes(file).value();
   }
 
-  /// The lines of a table, begun at their lower end, with what their rows say.
+  /// The lines of a table, starting at their lower end, with their rows.
   struct Row {
     Line line;
     std::map<std::string, std::string> values;
@@ -59,7 +59,8 @@ class InParts : public test::ScratchFolder {
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.line < b.line; });
     return rows;
   }
-  /// Closed branches may begin elsewhere: their places, and what does not depend on the direction.
+  /// Closed branches may begin elsewhere: compares their places, and values that do not depend on
+  /// the direction.
   static std::string difference(const Row& a, const Row& b) {
     for (const char* name : {"feature", "name", "height"})
       if (a.values.count(name) != b.values.count(name) ||
@@ -138,7 +139,7 @@ TEST_F(InParts, BranchesAreWhole) {
   }
 }
 
-/// The edges of an axis by what they hold, each from its lower end.
+/// The edges of an axis by their values, each from its lower end.
 auto graph_of(const MedialAxis& axis) {
   const auto key = [](const Disk& disk) {
     return std::array{disk.center.x, disk.center.y, disk.radius};

@@ -1,4 +1,4 @@
-// Readers: what goes in comes out, whatever the bytes are.
+// Readers: written data is read back, and no bytes break a reader.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -319,11 +319,11 @@ TEST_F(Io, APipeThatWasReadIsOpenedAgain) {
   EXPECT_EQ(document->items.size(), 1U);
 }
 
-/// Runs an action with a file as standard input and gives what it wrote to standard output.
+/// Runs an action with a file as standard input, and returns its standard output.
 std::string in_child(const std::string& input, const std::function<void()>& action) {
   int output[2];
   EXPECT_EQ(pipe(output), 0);
-  std::fflush(stdout);  // or the child writes what the tests before have printed
+  std::fflush(stdout);  // otherwise the child writes the output of earlier tests
   const pid_t child = fork();
   if (child == 0) {
     std::FILE* file = std::freopen(input.c_str(), "rb", stdin);

@@ -1,4 +1,5 @@
-// Writers: every format holds what it says, and no failure leaves half a file.
+// Writers: every file has the content that its format defines, and no failure leaves a partial
+// file.
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
@@ -278,7 +279,7 @@ TEST_F(Io, InterruptedWritesLeaveNothing) {
 
 // --------------------------------------------------------------------------------- read by GDAL
 
-/// What a program that knows nothing of medial finds in a file.
+/// The content that a program without knowledge of medial finds in a file.
 struct Layer {
   std::string name;
   std::vector<std::map<std::string, std::string>> rows;
@@ -388,7 +389,7 @@ TEST_F(Io, SpatialIndexesMadeLaterAreWholeAndFindWhatIsThere) {
       EXPECT_EQ(answer("SELECT rtreecheck('rtree_" + layer + "_geom')"), "ok");
       const auto indexed = [&] { return answer("SELECT count(*) FROM rtree_" + layer + "_geom"); };
       EXPECT_EQ(indexed(), std::to_string(features->GetFeatureCount()));
-      // What a window holds is the same by the index and feature by feature.
+      // A query by window gives the same features by the index and one by one.
       std::size_t inside = 0, found = 0;
       OGREnvelope window;
       window.MinX = 0.1, window.MaxX = 1.5, window.MinY = -0.3, window.MaxY = 0.4;
@@ -625,7 +626,7 @@ TEST_F(Io, PicturesDrawShortEdgesInFewPieces) {
   EXPECT_GT(lines(200, 0), 200U * 2);
 }
 
-/// What another program puts in its place meanwhile stays.
+/// A file that another program writes in its place meanwhile stays.
 TEST_F(Io, ANewFileForLayersReplacesNone) {
   const auto new_file = [this](const char* text) {
     Result<PendingFile> file = PendingFile::create(path("a.gpkg"));

@@ -30,7 +30,7 @@ double foot_parameter(const Site& site, Vec2 center) {
 
 double distance_to(const Site& site, Vec2 p) { return distance(foot(site, p), p); }
 
-/// What does not hold of the diagram of a polygon; empty where all does.
+/// A text about the properties that a polygon's diagram violates; empty if there are none.
 std::string check_diagram(const Shape& shape, const VoronoiDiagram& diagram) {
   const double slack = 1e-7 * diagonal(bounding_box(shape));
   const std::size_t holes = shape.hole_count(), outer = shape.loop_count() - holes;
@@ -201,7 +201,7 @@ TEST(LeeDiagram, LessItsSpokesIsTheAxis) {
   EXPECT_NEAR(length_of_edges, total_length(*axis), 1e-12);
 }
 
-/// What a bridge touches stands in the lists in pieces, and is one again in the end.
+/// The lists have a touched element in pieces, and the result has it in one piece again.
 std::string check_holes(const Rings& rings) {
   const Shape shape = built(rings);
   const auto diagram = voronoi_diagram(shape, {.threads = 1});

@@ -314,7 +314,7 @@ TEST(Load, FeaturesWithAnErrorOfTheirOwnAreLeftOut) {
   EXPECT_EQ(file.items, (std::vector<int>{0, 10, 20, 30, 40, 60, 70, 80, 90}));
   EXPECT_EQ(left_out, std::vector<std::string>{"left out: feature 15: nothing [empty]"});
 
-  // What would end all others, too, ends everything.
+  // An error that would stop all features stops everything.
   for (const ErrorCode code : {ErrorCode::cancelled, ErrorCode::out_of_memory,
                                ErrorCode::invalid_option, ErrorCode::internal}) {
     const auto stop = [&](std::size_t, int) -> Status { return Error{code, "stop", {}}; };

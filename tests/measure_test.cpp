@@ -424,7 +424,7 @@ TEST(LargestDisjointDisks, BeginWithTheDeepestOfTheAxis) {
       if (!image.ok()) continue;  // rotated or shifted, rings that touch may cross
       const auto found = largest_disjoint_disks(*image, 1);
       ASSERT_EQ(found.size(), 1U) << symmetry.name;
-      const double far = norm(image->points[0]);  // what its coordinates lost
+      const double far = norm(image->points[0]);  // the precision that its coordinates lost
       EXPECT_NEAR(found[0].radius, symmetry.scale() * disks[0].radius,
                   2e-14 * symmetry.scale() * size + 0x1p-50 * far)
           << symmetry.name;

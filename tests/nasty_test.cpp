@@ -564,7 +564,7 @@ INSTANTIATE_TEST_SUITE_P(Classes, NastyShapes, testing::ValuesIn(shapes),
 
 class NastyShapesByLee : public NastyShapes {};
 
-/// Where rounding decides what disks touch, `disks` computes the axis.
+/// If rounding decides what disks touch, `disks` computes the axis.
 TEST_P(NastyShapesByLee, HaveTheTrueGraphUnderAllSymmetries) {
   expect_at_most(GetParam(), faults(false, method::Lee{}));
 }

@@ -140,7 +140,7 @@ TEST(CircleOfArcs, OffBySomeTolerancesIsVerified) {
   }
 }
 
-/// What ties have contracted stays so where nearer ones would turn an edge around.
+/// Contracted ties stay contracted, even if closer ties would turn an edge around.
 TEST(CircleOfArcs, OfThousandsIsVerified) {
   constexpr double size = 3e-14;
   constexpr std::uint64_t seed = 10;
@@ -401,7 +401,7 @@ TEST(BarWithEndsOfArcs, OfTwoQuartersHasALeafInACentre) {
                   14);
 }
 
-/// Ties that are far coarser than rounding may join what is no tie.
+/// Ties that are far coarser than rounding may join nodes that are not ties.
 TEST(Gear, WithACoarseToleranceIsVerified) {
   const Ring gear{
       {{1, 0},

@@ -1,4 +1,4 @@
-// Packs: what comes back lies within the bound, and no bytes break the reader.
+// Packs: unpacked shapes are within the bound, and no bytes break the reader.
 #include "medial/pack.h"
 
 #include <gtest/gtest.h>

@@ -28,7 +28,7 @@ auto key_of(const Node& node) {
   return std::tuple(node.disk.center.x, node.disk.center.y, node.disk.radius, node.kind,
                     node.component);
 }
-/// Puts parts together; says what is wrong with one.
+/// Assembles parts; reports what is wrong with one.
 struct Joined {
   explicit Joined(const Shape& shape) { axis.sites = Problem(shape, options).result_sites(); }
 
@@ -72,7 +72,7 @@ struct Joined {
   }
 };
 
-/// The axis of a shape in parts of about so many nodes.
+/// The axis of a shape in parts of about this many nodes.
 Joined joined(const Shape& shape, std::size_t part_nodes, int threads = 1) {
   Joined joined(shape);
   joined.options.threads = threads;

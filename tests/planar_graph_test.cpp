@@ -106,7 +106,7 @@ std::string fault_of(const VoronoiDiagram& diagram) {
   return "";
 }
 
-/// What is wrong by both certificates: the one above and the library's own.
+/// The faults that both certificates find: the one above and the library's own.
 std::string fault_of(const PlanarGraph& planar_graph, const VoronoiDiagram& diagram) {
   const VoronoiCertificate certificate = verify(planar_graph, diagram, {.threads = 1});
   return certificate.passed ? fault_of(diagram) : "not verified: " + certificate.failures.front();
@@ -304,7 +304,7 @@ TEST(PlanarGraph, PointsAloneMayBeAsNearToEachOtherAsTheyLike) {
   EXPECT_TRUE(voronoi_diagram(*tiny, {.threads = 1}).ok());
 }
 
-/// However near, and once what is that near touches.
+/// At any distance, and once with a point so near that it touches.
 TEST(PlanarGraph, WhatIsNearBesideEdgesIsRight) {
   const std::uint64_t count = shape_count(166, 24);
   const auto expect_right = [](const PlanarGraph& planar_graph, std::uint64_t seed) {
@@ -530,7 +530,7 @@ TEST(PlanarGraph, NearestSiteIsTheOneByDistance) {
   EXPECT_EQ(SiteLocator({}).nearest({0, 0}).site, no_site);
 }
 
-/// A random planar graph without crossings: what would cross is left out.
+/// A random planar graph without crossings: leaves out edges that would cross.
 Chains random_planar_graph(std::uint64_t seed) {
   Random random(seed);
   const auto u = [&] { return uniform(random); };

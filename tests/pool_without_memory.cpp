@@ -1,4 +1,4 @@
-// What the pool does when memory runs out: a part of pool_tests alone, since it replaces `new`.
+// The pool when memory runs out: a part of pool_tests alone, since it replaces `new`.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ int failures(const Work& work) {
   return count;
 }
 
-/// Puts so many tasks at the same time.
+/// Adds this many tasks at the same time.
 void nest(int depth, const std::function<void()>& task) {
   if (depth > 0) in_parallel([&] { nest(depth - 1, task); }, task);
 }

@@ -262,7 +262,7 @@ TEST(PotentialField, TheTreeKeepsItsBound) {
   }
 }
 
-/// What lies far away adds as moments, so few of the charges are summed one by one.
+/// Distant charges are summed by moments, so few of the charges are summed one by one.
 TEST(PotentialField, AForceCostsLessThanAllCharges) {
   const Charges charges(border_of(maze(16000)));
   Evaluator evaluator(charges);
@@ -280,7 +280,7 @@ TEST(PotentialField, AForceCostsLessThanAllCharges) {
   EXPECT_LT(static_cast<double>(work) / forces, 0.4 * static_cast<double>(charges.size()));
 }
 
-/// What lies side by side is one set wherever the boundary comes to it.
+/// Adjacent charges form one set, wherever the boundary passes.
 TEST(PotentialField, AForceDoesNotDependOnTheOrderOfHoles) {
   std::vector<Charge> pieces;
   for (int i = 0; i < 2500; ++i) {

@@ -233,7 +233,7 @@ TEST(Potential, StartsOnTheExactAxisWhereLinesCostTooMuch) {
   ASSERT_TRUE(axis.ok());
   EXPECT_EQ(axis->statistics.queries, 0U);
   EXPECT_TRUE(verify(shape, *axis).passed);
-  // Whatever the threads: what they have done is counted, not the time.
+  // For any number of threads: their work is counted, not the time.
   const auto three = compute(shape, {.method = method::Potential{}, .threads = 3});
   ASSERT_TRUE(three.ok());
   ASSERT_EQ(three->nodes.size(), axis->nodes.size());
@@ -485,7 +485,7 @@ Rings slotted_disk(int slots) {
   return rings;
 }
 
-/// Coarse to fine leaves the teeth of a border out, and what it keeps is on the axis of the border.
+/// Coarse to fine omits the teeth of a boundary, and the rest is on the axis of the boundary.
 TEST(Potential, CoarseToFineLeavesSmallTeethOut) {
   Ring ring;
   Random random(3);

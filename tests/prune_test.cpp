@@ -115,7 +115,7 @@ TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
   EXPECT_GT(removed, 100U);
 }
 
-/// What is kept is the axis it was: the same curves, and disks that touch the boundary.
+/// The pruned part is unchanged: the same curves, and disks that touch the boundary.
 TEST(Prune, CutsEdgesExactly) {
   std::size_t cuts = 0;
   for (std::uint64_t seed = 0; seed < prune_count / 4; ++seed) {

@@ -1,4 +1,4 @@
-// Images: their topology, their exact distances, and brushfires, against what is obvious.
+// Images: their topology, their exact distances, and brushfires, compared with simple computations.
 
 #include "medial/raster.h"
 
@@ -235,7 +235,7 @@ void expect_outline(const Image& image) {
   ASSERT_TRUE(shape.ok()) << to_string(shape.error()) << text(image);
   EXPECT_EQ(area(*shape), static_cast<double>(image.count()));
   EXPECT_EQ(report.collinear_points + report.repeated_points, 0U);
-  // The interior is connected over sides only: what touches in a corner is another component.
+  // The interior is connected over sides only: pixels that touch at a corner are another component.
   EXPECT_EQ(shape->component_count(), count_parts(image, true, false)) << text(image);
 
   // Through necks it is connected as the image is.
@@ -317,7 +317,7 @@ void expect_smooth_outline(const Image& image) {
   ASSERT_TRUE(arcs.ok()) << to_string(arcs.error());
   const auto shape = build_shape(*arcs);
   ASSERT_TRUE(shape.ok()) << to_string(shape.error()) << text(image);
-  // Necks connect what touches in a corner: the shape has the image's own topology.
+  // Necks connect pixels that touch at a corner: the shape has the image's own topology.
   EXPECT_EQ((Topology{shape->component_count(), shape->hole_count()}), topology(image))
       << text(image);
 }

@@ -196,7 +196,7 @@ TEST(Rebuild, OfAPrunedAxisIsTheUnionOfItsDisks) {
   EXPECT_GT(smaller, shape_count / 8);
 }
 
-/// The measure `area` states what is lost.
+/// The measure `area` states the lost area.
 TEST(Rebuild, OneEndCutOffLosesTheAreaThatItsMeasureTells) {
   // A house: one roof corner of 90 degrees.
   const Case one = case_of({{0, 0}, {4, 0}, {4, 4}, {2, 6}, {0, 4}});
@@ -298,7 +298,7 @@ TEST(Rebuild, TangentsOfANearCircle) {
   }
 }
 
-/// The hull of two disks, and what more disks add to it.
+/// The hull of two disks, and the effect of more disks.
 TEST(Rebuild, HullsOfAFewDisks) {
   MedialAxis axis;
   axis.nodes = {{{{0, 0}, 2}}, {{{10, 0}, 1}}};

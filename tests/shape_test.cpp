@@ -371,7 +371,7 @@ TEST(Magnitudes, TinyAndHugeUnits) {
     const Box box = bounding_box(*shape);
     EXPECT_EQ(box.high, (Vec2{9 * unit, 9 * unit}));
     EXPECT_NEAR(diagonal(box) / unit, 9 * std::sqrt(2.0), 1e-14);
-    // The crossing of a bow tie, far beyond what a product of doubles holds.
+    // The crossing of a bow tie, far beyond the precision of a product of doubles.
     const std::vector<Ring> bow = {{{{0, 0}, {4 * unit, 4 * unit}, {4 * unit, 0}, {0, 4 * unit}}}};
     const Result<Shape> crossed = build_shape(bow);
     ASSERT_FALSE(crossed.ok());
@@ -543,7 +543,7 @@ TEST(Adversarial, VerticalEdgesAndEqualX) {
 
 // ------------------------------------------------------------------------------ small polygons
 
-/// What a ring becomes where another ring, far away, has the sweep decide.
+/// The result for a ring if another ring, far away, requires the sweep.
 Result<Shape> swept(const Ring& ring, ShapeReport& report) {
   const Ring far{{{1000, 1000}, {1001, 1000}, {1000, 1001}}};
   Result<Shape> shape = build_shape(std::vector<Ring>{ring, far}, {}, &report);

@@ -178,7 +178,7 @@ TEST(Sides, WhatIsTooSteepOrTooSharpIsIllegal) {
   EXPECT_FALSE(edge.strictly_legal(1e-12));
 }
 
-/// A pack's disks are off by its error: what that explains is not illegal, and more is.
+/// A pack's disks have its error: a violation that it explains is not reported, a larger one is.
 TEST(Sides, WhatAPacksErrorExplainsIsNotIllegal) {
   MedialAxis axis;
   axis.method = "pack";

@@ -1,4 +1,4 @@
-// Meshes to solids: what is joined, turned, nested, mended and refused; the predicates below.
+// Meshes to solids: joining, orienting, nesting, mending and refusing; the predicates below.
 
 #include <gtest/gtest.h>
 

@@ -90,7 +90,8 @@ TEST(Tiles, MakeTheSameOnAnyNumberOfThreads) {
   }
   ASSERT_EQ(report.size(), 4U);
   EXPECT_EQ(report[3].tiles, 64U);
-  // Of a maze each level passes on what its windows' borders cross: half of the level below.
+  // In a maze, each level passes on the edges that cross its windows' borders: half of the level
+  // below.
   for (std::size_t level = 0; level < 3; ++level) {
     EXPECT_LT(report[level].edges, report[level + 1].edges) << level;
     EXPECT_GT(report[level].edges, 0U) << level;

@@ -91,7 +91,7 @@ TEST(VerifyArcs, PassesAxesInClosedForm) {
   for (const HandMadeArcs& m : all_hand_made_arcs()) {
     const Certificate certificate = verify(m.shape, m.axis);
     EXPECT_TRUE(certificate.passed) << joined(certificate);
-    // A bound, with what rounding leaves open next to an arc's centre.
+    // A bound that includes the uncertainty next to an arc's centre.
     EXPECT_LE(certificate.largest_residual, 1e-13);
     EXPECT_LE(certificate.largest_uncovered, 2e-15);
     EXPECT_NEAR(certificate.disks_area, certificate.shape_area, 1e-14);
@@ -415,7 +415,7 @@ TEST(VerifyArcsFinds, ArcsInPlaceOfTheVertexAtTheirEnd) {
 }
 
 TEST(VerifyArcsFinds, DamageInComputedAxes) {
-  // The engine may be wrong here, so only what passes is damaged; but most must pass.
+  // The engine may be wrong here, so damage only axes that pass; but most must pass.
   unsigned passed = 0, tried = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
     const auto shape = build_shape(test::random_arc_shape(seed).rings);

@@ -175,7 +175,7 @@ TEST(VerifyFinds, AnyDroppedEdge) {
       HandMade damaged = m;
       damaged.axis.edges.erase(damaged.axis.edges.begin() + static_cast<std::ptrdiff_t>(i));
       damaged.finish();
-      // Between two vertices the disks of both ends cover what the edge's would.
+      // Between two vertices, the disks of both ends cover those of the edge.
       if (m.axis.edges[i].weight == 1)
         expect_failure(damaged, "which differs from the shape's area");
       const Certificate certificate = verify(damaged.shape, damaged.axis);
@@ -487,7 +487,7 @@ TEST(Verify, NeverCrashesOnRandomDamage) {
 }
 
 TEST(VerifyFinds, DamageInComputedAxes) {
-  // The engine may be wrong here, so only what passes is damaged; but most must pass.
+  // The engine may be wrong here, so damage only axes that pass; but most must pass.
   constexpr unsigned count = 150;
   unsigned passed = 0;
   for (unsigned seed = 0; seed < count; ++seed) {

@@ -23,7 +23,7 @@ struct Case {
   std::string name;
   std::vector<Ring> rings;
   std::optional<Error> error;
-  std::optional<bool> valid;  ///< what its file says, where it says so
+  std::optional<bool> valid;  ///< from its file, if stated there
 };
 
 inline std::vector<std::string> split(const std::string& line, char separator) {
@@ -94,7 +94,7 @@ inline std::vector<Case> read_segments(const std::filesystem::path& path) {
   return {one};
 }
 
-/// What any file holds, curves as arcs.
+/// The content of any file, with curves as arcs.
 inline std::vector<Case> read_cases(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   if (name.ends_with(".tsv")) return read_table(path);

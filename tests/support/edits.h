@@ -1,6 +1,6 @@
 #pragma once
 
-// Random edits of shapes, and what is wrong with an axis that follows them.
+// Random edits of shapes, and checks of an axis that follows them.
 
 #include <cstdint>
 #include <optional>
@@ -15,7 +15,7 @@ namespace medial::test {
 /// certificate refuses of both is not the editor's fault.
 std::string fault_of(const Editor& editor);
 
-/// What random edits change: vertices alone, also whole loops, or also loops and bulges.
+/// The kinds of random edits: of vertices alone, also of whole loops, or also of loops and bulges.
 enum class EditKinds : std::uint8_t { vertices, loops, arcs };
 
 /// A small shape, with holes or without; not of every seed a valid one.

@@ -10,7 +10,7 @@
 
 namespace medial::test {
 
-/// Whether sanitizers watch: what takes a second otherwise may take twenty then.
+/// Whether sanitizers are on: a task of a second may then take twenty.
 #ifdef MEDIAL_SANITIZED
 inline constexpr bool sanitized = true;
 #else

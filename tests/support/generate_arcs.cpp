@@ -120,7 +120,7 @@ Rings bent(Random& random, const Rings& rings, double keep_straight, double slig
     for (std::size_t i = 0; i < n; ++i) {
       const Vec2 a = points[i];
       const Vec2 b = points[(i + 1) % n];
-      // Each of two edges may use four tenths of what lies between them.
+      // Each of two edges may use 0.4 of the gap between them.
       double clearance = std::numeric_limits<double>::infinity();
       for (const Ring& other : rings) {
         const std::size_t m = other.points.size();

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the generators of shapes share.
+// Shared by the generators of shapes.
 
 #include <cmath>
 #include <numbers>

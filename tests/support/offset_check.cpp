@@ -64,7 +64,7 @@ Vec2 some_point(const Ring& ring) {
   return verify_detail::point_at(first, share * verify_detail::length_of(first));
 }
 
-/// What is wrong with a region, if anything.
+/// A text about what is wrong with a region; empty if nothing is.
 std::string fault_of(const Offsets& offsets, std::size_t i) {
   const OffsetRegion& region = offsets.regions[i];
   if (region.rings.empty()) return "a region without rings";
@@ -368,7 +368,7 @@ PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pix
     for (const RowRun& run : runs)
       if (run.far) (run.in ? far_in : far_out).push_back(run.set);
   }
-  // What pixels break off at the tip of a cusp is nowhere far from the curve.
+  // The part that pixels cut off at the tip of a cusp is close to the curve.
   const auto count_sets = [&](std::vector<std::uint32_t>& far) {
     for (std::uint32_t& set : far) set = sets.find(set);
     std::ranges::sort(far);

@@ -1,6 +1,6 @@
 #pragma once
 
-// What must hold for offset curves, measured without the axis.
+// Properties of offset curves, measured without the axis.
 
 #include <span>
 #include <string>
