@@ -1,5 +1,5 @@
-// medial_bench_edits: how long medial::Editor takes to repair an axis when one vertex moves, beside
-// computing the axis; one thread, processor time. Prints Markdown.
+// medial_bench_edits: the time in which medial::Editor repairs an axis when one vertex moves,
+// compared with computing the axis; one thread, processor time. Prints Markdown.
 //
 //   medial_bench_edits [EDITS] [SHARE]     (default: 2000 edits of each shape, 0.33)
 //

@@ -1,5 +1,5 @@
-// medial_bench_offsets: ten offset curves of one polygon beside GEOS's buffers; one thread, best of
-// some rounds, processor time. Prints Markdown.
+// medial_bench_offsets: ten offset curves of one polygon, compared with GEOS's buffers; one thread,
+// best of several rounds, processor time. Prints Markdown.
 //
 //   medial_bench_offsets [FILE]     (default: the coastline of New Guinea)
 

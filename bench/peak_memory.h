@@ -10,7 +10,7 @@
 
 namespace medial::bench {
 
-/// The largest memory that is resident from here on, above what is resident now. Linux only;
+/// The peak of resident memory from here on, above the memory that is resident now. Linux only;
 /// elsewhere 0.
 class PeakMemory {
  public:

@@ -76,7 +76,7 @@ Points blob(std::size_t count) {
   return points;
 }
 
-/// A star; of needles no two are alike.
+/// A star; no two needles are equal.
 Points needles(std::size_t count, bool alike, std::mt19937_64& random) {
   std::uniform_real_distribution<double> share(0, 1);
   Points points;

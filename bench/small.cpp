@@ -45,7 +45,7 @@ Shapes footprints() {
   return all;
 }
 
-/// Microseconds for each of `count` things.
+/// Microseconds for each of `count` items.
 double least(std::size_t count, const std::function<void()>& work) {
   double best = 0;
   for (int round = 0; round < 5; ++round) {
@@ -61,7 +61,7 @@ struct Steps {
   bool axis = true, verify = false;
 };
 
-/// How many come out, verified where that is asked for.
+/// 1 if all steps succeed, else 0.
 std::size_t run(const std::vector<Ring>& rings, const Steps& steps) {
   const auto shape = medial::build_shape(rings);
   if (!shape || !steps.axis) return shape.ok() ? 1 : 0;

@@ -1,4 +1,4 @@
-// How many times as fast an axis is on as many cores as there may be, by a model.
+// The speed of an axis on any number of cores, relative to one, by a model.
 //
 //     medial_bench_threads [--quick]
 //
@@ -42,7 +42,7 @@ class Span {
     seconds_ += now - std::exchange(last_, now);
     return seconds_;
   }
-  /// What follows has to wait for the first `seconds` only.
+  /// The following work must wait only for the first `seconds`.
   void go_to(double seconds) {
     last_ = processor_seconds();
     seconds_ = seconds;
@@ -55,7 +55,7 @@ class Span {
 
 Span span;
 
-/// Parts that all begin where this is made and of which none has to wait for another.
+/// Parts that all begin at the creation of this object, and do not wait for each other.
 class Fork {
  public:
   template <class Part>

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the experiments of the papers share: what a run asks for, the clock, files, fits.
+// Shared by the experiments of the papers: the options of a run, the clock, files, fits.
 
 #include <algorithm>
 #include <filesystem>
@@ -45,7 +45,7 @@ Status in_order(Steps&&... steps) {
 
 using bench::processor_seconds;
 
-/// Runs work() some times, or once where it fails or takes a minute; keeps the last result and the
+/// Runs work() several times, or once if it fails or takes a minute; keeps the last result and the
 /// least time.
 template <class Work>
 auto timed(int rounds, double& least, const Work& work) {

@@ -21,7 +21,7 @@ class Figure {
   explicit Figure(Box box);
 
   void pen(double red, double green, double blue, double line_width);
-  /// One of nine colours, for what has to be distinguished by a number.
+  /// One of nine colours, to distinguish numbered items.
   void color(std::size_t which, double line_width);
   void ink() { pen(0.15, 0.15, 0.17, 1.2); }
   void thin() { pen(0.6, 0.6, 0.63, 0.8); }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fails, naming the places, if a source is not in the house's format (`make format` mends it).
+# Fails if a source is not formatted, and lists the places (`make format` formats it).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 find include src cli papers tests bench examples -name '*.h' -o -name '*.cpp' | sort |

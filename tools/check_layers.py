@@ -30,9 +30,9 @@ LAYERS = {
 }
 ORDER = list(LAYERS)
 LAYER_OF_HEADER = {f"medial/{name}.h": layer for layer, names in LAYERS.items() for name in names}
-# The certificate must not repeat an engine's mistakes: of the layers below it, it uses these alone.
+# The certificate must not repeat an engine's mistakes: it uses only these files of the layers below it.
 SHARED_WITH_VERIFY = ("base/", "shape/", "axis/", "verify/", "medial/", "site/joint.h")
-# Of src/io, what needs a library that neither Python nor browsers have; the rest is the layer `text`.
+# The files of src/io that need libraries which Python and browsers lack; the rest is the layer `text`.
 BEYOND_TEXT = re.compile(r"io/(gis/|pictures/|formats/(dxf|font|pack|assimp))")
 LIBRARIES_OF_TEXT = re.compile(r"(svgpp|libxml|simdjson|nlohmann/|zlib\.h)")
 IO_ONLY = re.compile(r"(gdal|ogr|cpl_|geos|cairo|png\.h|svgpp|libxml|dl_|ft2build|simdjson|nlohmann/|CLI/|zlib\.h|assimp|shapefil\.h)", re.IGNORECASE)

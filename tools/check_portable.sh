@@ -1,8 +1,8 @@
 #!/bin/bash
-# Reads the sources of the core with compilers that other faces of the library need: clang 14 with its
-# libc++, emscripten (32 bits, libc++ 13), and g++ for 32 bits. What is not installed is left out.
-# clang reads one source at a time, so that none lacks an include; the others read eight of a folder at
-# a time, as cmake/unity.cmake has it.
+# Parses the sources of the core with the compilers of other builds: clang 14 with its libc++, emscripten
+# (32 bits, libc++ 13), and g++ for 32 bits. Skips compilers that are not installed. clang reads each source
+# alone, which finds missing includes; the others read eight sources of a folder at a time, like unity builds
+# (cmake/unity.cmake).
 # usage: tools/check_portable.sh [jobs]
 cd "$(dirname "$0")/.." || exit 1
 jobs=${1:-$(nproc)}
@@ -18,7 +18,7 @@ for source in $(sort <<< "$sources"); do
 done
 status=0
 
-# check NAME SOURCES COMMAND...: reads the sources with a compiler, if it is there and works.
+# check NAME SOURCES COMMAND...: parses the sources with a compiler, if it is installed and works.
 check() {
   local name=$1 files=$2
   shift 2

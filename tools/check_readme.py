@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Checks that what the documents say holds.
+"""Checks the statements of the documents.
 
     tools/check_readme.py PROGRAM
 
-Runs the `medial` commands of every page's sh blocks, and those of the manual's examples, in a scratch folder
-with data/, page by page in their order. Looks for what the pages link to and cite, for the paths that they
-name, for the `make` targets, and for the functions and options that ARCHITECTURE.md and the pages in docs name;
-compares the manual with `--help-all`, and README.md's C++ with the example that the install test builds; counts
-the words of the pages in docs.
+Runs the `medial` commands of every page's sh blocks, and of the manual's examples, page by page in order, in a
+scratch folder with data/. Checks that links, citations, paths and `make` targets exist, and the functions and
+options that ARCHITECTURE.md and the pages in docs name; compares the
+manual with `--help-all`, and README.md's C++ with the example that the install test builds; counts the words of the pages in docs.
 """
 
 import concurrent.futures
@@ -49,7 +48,7 @@ def faults_of_commands(page, program):
         os.symlink(pathlib.Path(program).resolve(), pathlib.Path(scratch) / "medial")
         environment = dict(os.environ, PATH=scratch + os.pathsep + os.environ["PATH"])
         for command in commands_of(page):
-            # Of a pipe, every part but one that `head` cuts short has to succeed.
+            # Every part of a pipe must succeed, except one that `head` cuts short.
             pipe = "" if "| head" in command else "set -o pipefail; "
             done = subprocess.run(["bash", "-c", pipe + command], cwd=scratch, env=environment, text=True,
                                   capture_output=True, check=False)
@@ -105,7 +104,7 @@ def faults_of_length(page):
 
 
 def expanded(path):
-    """Every path that braces stand for: a/{b,c}.h is a/b.h and a/c.h."""
+    """Expands braces in paths: a/{b,c}.h is a/b.h and a/c.h."""
     parts = [re.split(",", part[1:-1]) if part.startswith("{") else [part]
              for part in re.findall(r"\{[^}]*\}|[^{}]+", path)]
     return ["".join(choice) for choice in itertools.product(*parts)]
@@ -121,7 +120,7 @@ def faults_of_paths(page):
 
 
 def faults_of_layers(page):
-    """The table of layers against the one that tools/check_layers.py checks."""
+    """Compares the table of layers with that of tools/check_layers.py."""
     layers = re.findall(r'^    "(\w+)": \[', (ROOT / "tools" / "check_layers.py").read_text(), re.MULTILINE)
     listed = re.findall(r"^\| `(\w+)` \|", page.read_text().split("## Layers")[1], re.MULTILINE)
     return [] if listed == [layer for layer in layers if layer != "all"] else ["the layers are not those of check_layers.py"]

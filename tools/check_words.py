@@ -3,7 +3,7 @@
 
     tools/check_words.py [PATH...]
 
-Reads documents whole, and of sources the comments and strings only. Without paths: every file that git
+Reads whole documents, and only the comments and strings of sources. Without paths, reads every file that git
 tracks. Prints one line per fault, with what to write instead.
 """
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The documentation as a static site, with the gallery of notebooks that are run for it.
+# Builds the documentation as a static site, and runs the notebooks of its gallery.
 #
 #   tools/docs.sh gallery FOLDER    run the notebooks with the environment's Python: out/docs/gallery
 #   tools/docs.sh site FOLDER       the whole site: out/docs

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Builds all with clang 14, coverage and sanitizers, and lets libFuzzer find shapes, edits and files that end
-# with `internal`, are not verified, or crash; and edits whose axis is not that of compute(). What it found
-# stays in TREE/found-NAME.
+# Builds everything with clang 14, coverage and sanitizers. Lets libFuzzer search for shapes, edits and files that
+# end with `internal`, are not verified, or crash, and for edits whose axis differs from that of compute(). Keeps
+# the inputs that it finds in TREE/found-NAME.
 # usage: tools/fuzz_coverage.sh TREE JOBS SECONDS
 cd "$(dirname "$0")/.." || exit 1
 tree=$1 jobs=$2 seconds=$3

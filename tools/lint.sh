@@ -3,7 +3,7 @@
 #
 #   tools/lint.sh TREE JOBS
 #
-# It reads the sources of a unity build, so that each folder's headers are read a few times only:
+# Reads the sources of a unity build, which reads each folder's headers only a few times: it takes
 # minutes instead of hours.
 set -euo pipefail
 tree=$1

@@ -3,8 +3,8 @@
 
     tools/make_examples.py [FOLDER]     (data/ of the project by default)
 
-The first three are one polygon with holes each, as well-known text; the plate is a DXF drawing of
-lines, arcs and circles. The same folder comes out every time.
+Each of the first three is one polygon with holes, as well-known text; the plate is a DXF drawing of
+lines, arcs and circles. Every run writes the same files.
 """
 
 import math

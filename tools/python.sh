@@ -2,14 +2,14 @@
 # The Python package in an environment of its own.
 #
 #   tools/python.sh environment FOLDER    make it, with the packages that tests and notebooks use
-#   tools/python.sh options FOLDER        what CMake needs to build the package, if it has nanobind
+#   tools/python.sh options FOLDER        print CMake's options for building the package, if it has nanobind
 #   tools/python.sh install FOLDER TREE   put the package, built in TREE, into it
 #   tools/python.sh test FOLDER TREE      install it; run tests, examples and the check of types
 #   tools/python.sh spark FOLDER TREE     install it beside Spark, Dask and DuckDB, in FOLDER; run their tests
 #   tools/python.sh bench-spark FOLDER TREE  the same, beside GSHHG; measure Spark
 #   tools/python.sh leaks FOLDER TREE     install it; a million calls, which may not take more memory
 #
-# `test` ends with status 77, which counts as skipped, where the environment cannot be made.
+# `test` exits with status 77, which counts as skipped, if the environment cannot be made.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 task=$1 folder=$2 tree=${3:-}
@@ -19,7 +19,7 @@ wished="shapely geopandas pyarrow networkx scipy igraph matplotlib scikit-image 
 
 environment() {
   [ -x "$folder/bin/python" ] || "$python" -m venv "$folder" || return 1
-  # Each wished package alone: one that cannot be had leaves the others.
+  # Installs optional packages one by one: if one is not available, the others still are.
   "$folder/bin/python" -m pip install --quiet --disable-pip-version-check $needed || return 1
   "$folder/bin/python" -m pip install --quiet --disable-pip-version-check $wished ||
     for package in $wished; do
@@ -28,7 +28,7 @@ environment() {
     done
 }
 
-# The packages that bring an engine, and from Maven what Sedona needs, if it can be had.
+# The packages that contain an engine, and Sedona's dependencies from Maven, if available.
 engines() {
   [ -x "$folder/bin/python" ] || "$python" -m venv "$folder"
   "$folder/bin/python" -m pip install --quiet --disable-pip-version-check numpy pytest pyspark==4.0.1 \

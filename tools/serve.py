@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Serves a folder on 127.0.0.1, isolated from other sites: so its pages may use threads.
+"""Serves a folder on 127.0.0.1, isolated from other sites, so that its pages may use threads.
 
     tools/serve.py FOLDER [PORT]
 """

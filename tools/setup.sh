@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs from Debian's packages what is missing of the named groups in tools/packages.txt.
+# Installs the missing Debian packages of the named groups in tools/packages.txt.
 #
 #   tools/setup.sh [GROUP...]     without a group: build and test
 #

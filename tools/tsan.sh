@@ -3,8 +3,8 @@
 #
 #   tools/tsan.sh TREE JOBS
 #
-# The sanitizer has to see what orders the threads, so oneTBB is built with it as well, from the
-# source of Debian's package. With the installed oneTBB every task looks like a race.
+# The sanitizer must see how threads synchronize, so oneTBB is built with it, too, from the source of
+# Debian's package. With the installed oneTBB every task looks like a race.
 set -euo pipefail
 tree=$(mkdir -p "$1" && realpath "$1")
 jobs=$2

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Unpacks a Debian package that cannot be installed beside what is installed.
+# Unpacks a Debian package that conflicts with an installed one.
 #
 #   tools/unpack.sh PACKAGE FOLDER     does nothing if FOLDER is there already
 set -euo pipefail

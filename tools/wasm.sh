@@ -6,14 +6,14 @@
 #   tools/wasm.sh test TREE          run the tests in Node and, where it is installed, in Chromium
 #   tools/wasm.sh frames TREE        count frames while a vertex is dragged, in Chromium
 #
-# `build` and `test` end with status 77, which counts as skipped, where emscripten is missing.
+# `build` and `test` exit with status 77, which counts as skipped, if emscripten is missing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 task=$1 tree=$2
 npm="$tree/npm"
 
-# em++ for CMake. Boost's headers are linked into a folder where they are alone: the system's other
-# headers would shadow those of emscripten.
+# em++ for CMake. Boost's headers are linked into a folder of their own: the system's other headers
+# would shadow emscripten's.
 configure() {
   mkdir -p "$tree/headers"
   ln -sfn /usr/include/boost "$tree/headers/boost"
@@ -24,7 +24,7 @@ configure() {
     -DMEDIAL_UNITY="${UNITY:-ON}" > /dev/null
 }
 
-# What npm has for the studio and the tests; what needs it does without where it cannot be had.
+# The npm packages for the studio and the tests; both work without them if they are not available.
 packages() {
   command -v npm > /dev/null || return 1
   mkdir -p "$npm"
@@ -45,7 +45,7 @@ for (const path of paths) writeFileSync(path, with_memory(readFileSync(path), fa
 END
 }
 
-# Divides the module into what js/profile.mjs calls, which a page loads first, and the rest.
+# Divides the module into the functions that js/profile.mjs calls, which a page loads first, and the rest.
 divide() {
   cp "$1" "$2/medial.wasm"
   command -v wasm-split > /dev/null || { for_one_thread "$2" "$2/medial.wasm"; return; }

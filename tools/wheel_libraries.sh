@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the wheels of the Python package are made with: a compiler that links to an old glibc, zig from
-# PyPI, and the libraries that become part of them, static, from Debian's sources.
+# Prepares the build of the Python package's wheels: zig from PyPI, a compiler that links to an old glibc, and
+# the libraries that the wheels contain, built as static libraries from Debian's sources.
 #
 #   tools/wheel_libraries.sh FOLDER [GLIBC]    FOLDER/toolchain.cmake, FOLDER/prefix; done once
 set -euo pipefail
@@ -28,11 +28,11 @@ set(CMAKE_RANLIB $folder/bin/ranlib)
 set(CMAKE_PREFIX_PATH $prefix)
 set(CMAKE_FIND_USE_CMAKE_SYSTEM_PATH OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-# Debian's Boost asks for what newer standard libraries have removed.
+# Debian's Boost uses features that newer standard libraries have removed.
 set(CMAKE_CXX_FLAGS_INIT -DBOOST_NO_CXX98_FUNCTION_BASE)
 TOOLCHAIN
 
-# Headers alone: linked into a folder of their own, as those of the system's glibc would go before zig's.
+# Links only these headers into a folder of their own: the headers of the system's glibc would precede zig's.
 for headers in boost exboost svgpp fast_float nlohmann; do ln -sfn "/usr/include/$headers" "$prefix/include/$headers"; done
 mkdir -p "$prefix/lib/cmake/nlohmann_json"
 cat > "$prefix/lib/cmake/nlohmann_json/nlohmann_jsonConfig.cmake" <<CONFIG
@@ -40,7 +40,7 @@ add_library(nlohmann_json::nlohmann_json INTERFACE IMPORTED)
 target_include_directories(nlohmann_json::nlohmann_json INTERFACE $prefix/include)
 CONFIG
 
-# Debian's sources, of the release that runs here, without a change to the system's list of them.
+# Debian's sources of the installed release, without a change to the system's list of sources.
 release=$(. /etc/os-release && echo "$VERSION_CODENAME")
 echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian $release main" \
   > "$folder/apt/sources.list"
@@ -59,7 +59,7 @@ library() {
   mkdir -p "$folder/source/$package"
   (cd "$folder/source/$package" && apt source --download-only "$package" > /dev/null &&
     tar xf "$(find . -name '*.orig.tar.*' ! -name '*.asc' | head -1)" --strip-components=1)
-  # What Debian leaves out of zlib, and its CMakeLists.txt names.
+  # A file that zlib's CMakeLists.txt names, but Debian's package lacks.
   [ "$package" != zlib ] || { mkdir "$folder/source/zlib/win32" && touch "$folder/source/zlib/win32/zlib1.rc"; }
   cmake -S "$folder/source/$package" -B "$folder/source/$package/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake" -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR=lib \

