@@ -5,8 +5,8 @@
 
 Runs the `medial` commands of every page's sh blocks, and of the manual's examples, page by page in order, in a
 scratch folder with data/. Checks that links, citations, paths and `make` targets exist, and the functions and
-options that ARCHITECTURE.md and the pages in docs name; compares the
-manual with `--help-all`, and README.md's C++ with the example that the install test builds; counts the words of the pages in docs.
+options that ARCHITECTURE.md and the pages in docs name; compares the manual with `--help-all`, and README.md's
+C++ with the example that the install test builds; counts the words of the pages in docs.
 """
 
 import concurrent.futures
