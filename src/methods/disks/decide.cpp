@@ -83,7 +83,10 @@ bool Decider::decide_exactly(Step& step, const Disk& from) {
     if (both_pass(span, event)) return false;
     lose(span, event.site);
   }
-  if (!found) return false;
+  if (!found) {
+    if (is_exact) event = EventSearch(contacts_, span, from).next();
+    return is_exact;
+  }
   Span ahead = span;
   stay_on_pieces(asked, found->disk.center, ahead);
   const bool passes = ahead.right != span.right || ahead.left != span.left;
