@@ -310,18 +310,19 @@ double ends_stray(const Site& a, const Site& b, const Disk& from, const Disk& to
 /// The deviation that an edge may have: a few roundings of local coordinates.
 constexpr double few_roundings = 0x1p-50;
 
-/// The control point of an edge of two convex arcs that lie on one circle up to a few roundings.
-/// The edge is a hyperbola with foci at that small distance: either a straight line from the
+/// The control point of an edge of two convex arcs that lie on one circle up to less than verify()
+/// sees. The edge is a hyperbola with foci at that small distance: either a straight line from the
 /// centre, or a line to the centre and another one away from it, with a bend closer to the centre
-/// than rounding. Empty for other edges, whose control point can be computed accurately.
+/// than that. (Any other way past the centre touches both circles, too, but not both arcs.) Empty
+/// for other edges, whose control point can be computed accurately.
 std::optional<Control> control_at_common_centre(const Site& a, const Site& b, const Disk& from,
                                                 const Disk& to) {
-  constexpr double rounding = 0x1p-52;
+  constexpr double rounding = 0x1p-52, apart = 0x1p-47;
   if (!(a.curvature > 0 && b.curvature > 0)) return std::nullopt;
   const double radius = 1 / a.curvature, other_radius = 1 / b.curvature;
   const Vec2 centre = focus_of(a), other_centre = focus_of(b);
-  if (std::abs(radius - other_radius) > 2 * few_roundings ||
-      squared_norm(other_centre - centre) > 4 * few_roundings * few_roundings)
+  if (std::abs(radius - other_radius) > apart ||
+      squared_norm(other_centre - centre) > apart * apart)
     return std::nullopt;
   const Control straight{middle_of(from, to), 1};
   if (deviation(straight, a, b, from, to, true) <= few_roundings + ends_stray(a, b, from, to))
