@@ -26,7 +26,8 @@ using site::Site;
 /// dependency differ by no more than its square.
 constexpr double steepest = 0x1p24;
 
-/// Contacts that belong to a node of many arcs may be so many tolerances off.
+/// Contacts that belong to a node of many arcs may be so many tolerances off before it is put
+/// right.
 constexpr double hub_reach = 4;
 
 /// How near to each other, in tolerances, what becomes one node has to be: the sites of the two
@@ -57,6 +58,7 @@ class Merger {
         graph_(graph) {}
 
   void merge() {
+    if (boundary_.has_arcs) put_right();
     std::vector<std::uint32_t> open = candidates();
     if (open.empty()) return;
     collect_nodes(open);
@@ -79,6 +81,30 @@ class Merger {
   }
 
  private:
+  /// Beside arcs, the walk takes what one of its disks touches within the tolerance for one node,
+  /// from disk to disk: such a node moves to where it touches all its sites, if it does not
+  /// yet. (All of an arc that its disk nearly touches it need not touch.)
+  void put_right() {
+    const WorkVector<std::uint8_t> degree = degrees_of(graph_);
+    const auto is_hub = [&](std::uint32_t node) { return degree[node] > 3; };
+    link_ends(numbers_where(graph_.edges.size(), [&](std::size_t e) {
+      const auto [from, to] = graph_.edges[e].node;
+      return is_hub(from) || is_hub(to);
+    }));
+    for (std::uint32_t node = 0; node < graph_.nodes.size(); ++node) {
+      if (!is_hub(node)) continue;
+      Disk& disk = graph_.nodes[node].disk;
+      const std::vector<Touch> touched = contacts_of(node);
+      if (ranges::all_of(touched, [&](const Touch& one) {
+            return std::abs(site::gap(boundary_.sites[one.site], disk)) <= tolerance_;
+          }))
+        continue;
+      TieFit fit(tie_sites_, disk);
+      if (fit.fits(touched, tolerance_) && is_empty(fit.disk, graph_.nodes[node].component))
+        disk = fit.disk;
+    }
+  }
+
   /// What double may leave open when it looks for candidates.
   double bound() const { return 1.25 * nearnesses[0].level * tolerance_; }
 
