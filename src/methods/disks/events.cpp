@@ -245,7 +245,10 @@ Event EventSearch::first_contact(Event event) {
   // Every round comes earlier, but one that looked beyond and those that grow; rounding could make
   // rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
-    if (is_in_point(event)) return {};
+    if (is_in_point(event)) {
+      if (boundary_.sides == Sides::both) return {};  // where edges meet, no foot passes on
+      break;
+    }
     const bool is_contact = event.kind == Event::Kind::contact;
     const bool asks_part = std::exchange(is_slow, false) && is_contact;
     Event asked = asks_part                   ? part_of_way(empty, event)
