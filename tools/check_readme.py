@@ -45,6 +45,7 @@ def faults_of_commands(page, program):
     faults = []
     with tempfile.TemporaryDirectory() as scratch:
         os.symlink(ROOT / "data", pathlib.Path(scratch) / "data")
+        os.mkdir(pathlib.Path(scratch) / "out")
         os.symlink(pathlib.Path(program).resolve(), pathlib.Path(scratch) / "medial")
         environment = dict(os.environ, PATH=scratch + os.pathsep + os.environ["PATH"])
         for command in commands_of(page):
