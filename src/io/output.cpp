@@ -81,9 +81,13 @@ Result<fs::path> through_links(const std::string& path) {
   return resolved;
 }
 
+/// The mode of hidden folders. The sticky bit, which has no other use where nobody else may write,
+/// marks them as medial's: a user's own folder of that name is never removed.
+constexpr mode_t hidden_mode = S_ISVTX | S_IRWXU;
+
 /// Locks a hidden folder. The descriptor that holds the lock; or -1 with errno: EWOULDBLOCK where a
 /// process that lives holds it, ENOENT where there is no such folder any more, EPERM where it is
-/// not this user's alone.
+/// not one that medial has made for this user.
 int lock_folder(const std::string& folder) {
   const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (lock < 0) return -1;
@@ -94,7 +98,7 @@ int lock_folder(const std::string& folder) {
         lstat(folder.c_str(), &there) != 0)
       return errno;
     if (locked.st_ino != there.st_ino || locked.st_dev != there.st_dev) return ENOENT;
-    return locked.st_uid == geteuid() && (locked.st_mode & 0077U) == 0 ? 0 : EPERM;
+    return locked.st_uid == geteuid() && (locked.st_mode & 07777U) == hidden_mode ? 0 : EPERM;
   }();
   if (problem == 0) return lock;
   ::close(lock);
@@ -130,7 +134,7 @@ std::optional<HiddenFolder> make_hidden_folder(const fs::path& parent) {
   const std::string prefix = (parent / folder_prefix()).string();
   for (int number = 0;;) {
     const std::string path = prefix + std::to_string(number);
-    if (mkdir(path.c_str(), 0700) == 0) {
+    if (mkdir(path.c_str(), hidden_mode) == 0) {
       const int lock = lock_folder(path);
       if (lock >= 0 || (errno != EWOULDBLOCK && errno != ENOENT)) return HiddenFolder{path, lock};
       ++number;  // another process took it for a dead one
@@ -227,10 +231,15 @@ Status PendingFile::commit() {
     return lower_case(file.string()) == named;
   };
   std::partition(files.begin(), files.end(), std::not_fn(is_named));
+  const auto place_of = [&](const fs::path& file) {
+    return is_named(file) ? fs::path(target_) : fs::path(target_).replace_filename(file.filename());
+  };
+  // Before the first file is replaced: else old and new companions would be mixed.
+  for (const fs::path& file : files)
+    if (fs::is_directory(place_of(file), code)) return unwritable(target_, EISDIR);
   const Uninterrupted uninterrupted;
   for (const fs::path& file : files) {
-    const fs::path place =
-        is_named(file) ? fs::path(target_) : fs::path(target_).replace_filename(file.filename());
+    const fs::path place = place_of(file);
     inherit_permissions(file, place);
     fs::rename(file, place, code);
     if (code) return unwritable(target_, code.value());

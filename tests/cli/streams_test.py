@@ -169,6 +169,10 @@ class Interruption(CommandLine):
         os.chmod(self.path(hidden), 0o755)
         self.succeed("axis", "comb.wkt", "-o", "out.csv")
         self.assertIn(hidden, self.files())
+        # Nor is one that the user made, even for files of its own.
         os.chmod(self.path(hidden), 0o700)
+        self.succeed("axis", "comb.wkt", "-o", "out.csv")
+        self.assertIn(hidden, self.files())
+        os.chmod(self.path(hidden), 0o1700)
         self.succeed("axis", "comb.wkt", "-o", "out.csv")
         self.assertEqual(self.files(), ["comb.wkt", "out.csv"])
