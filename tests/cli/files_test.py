@@ -231,6 +231,17 @@ class Files(CommandLine):
         for preview in ("p.png", "./p.png"):
             self.refuse("invalid_option", "carve", "a.wkt", "--angle", "60", "-o", "p.png", "--preview", preview)
 
+    def test_companions_are_replaced_together(self):
+        self.write("a.wkt", RECTANGLE)
+        self.write("b.wkt", FRAME)
+        self.succeed("axis", "a.wkt", "-o", "s.shp")
+        os.remove(self.path("s.cpg"))
+        os.mkdir(self.path("s.cpg"))
+        parts = ["s.dbf", "s.shp", "s.shx"]
+        before = [self.read(part) for part in parts]
+        self.refuse("unwritable", "axis", "b.wkt", "-o", "s.shp")
+        self.assertEqual([self.read(part) for part in parts], before)
+
     def test_shapefiles_keep_letters(self):
         names = ["\u9ec4\u6cb3", "\u0394\u03ad\u03bb\u03c4\u03b1"]
         self.write("a.geojson", json.dumps({"type": "FeatureCollection", "features": [
