@@ -136,7 +136,14 @@ std::optional<HiddenFolder> make_hidden_folder(const fs::path& parent) {
     const std::string path = prefix + std::to_string(number);
     if (mkdir(path.c_str(), hidden_mode) == 0) {
       const int lock = lock_folder(path);
-      if (lock >= 0 || (errno != EWOULDBLOCK && errno != ENOENT)) return HiddenFolder{path, lock};
+      if (lock >= 0) return HiddenFolder{path, lock};
+      if (const int problem = errno;
+          problem == EMFILE || problem == ENFILE || problem == ENOMEM) {  // others could lock it
+        rmdir(path.c_str());
+        errno = problem;
+        return std::nullopt;
+      }
+      if (errno != EWOULDBLOCK && errno != ENOENT) return HiddenFolder{path, -1};
       ++number;  // another process took it for a dead one
     } else if (errno != EEXIST) {
       return std::nullopt;

@@ -85,7 +85,7 @@ Status check_free(GDALDataset& dataset, const std::string& name) {
       "SELECT type, name FROM sqlite_master WHERE name = {} COLLATE NOCASE", quoted(name, '\''));
   OGRLayer* found = dataset.ExecuteSQL(sql.c_str(), nullptr, nullptr);
   if (found == nullptr) return success();
-  const OGRFeatureUniquePtr row(found->GetNextFeature());
+  OGRFeatureUniquePtr row(found->GetNextFeature());
   Status free = success();
   if (row)
     free = Error{ErrorCode::unwritable,
@@ -93,6 +93,7 @@ Status check_free(GDALDataset& dataset, const std::string& name) {
                              "--output-layer gives the new layer another name",
                              row->GetFieldAsString(1), row->GetFieldAsString(0)),
                  {}};
+  row.reset();  // before the result that it came from
   dataset.ReleaseResultSet(found);
   return free;
 }
@@ -304,8 +305,9 @@ Status check_layer_name(const Target& target) {
   const auto refuse = [](std::string text) {
     return Error{ErrorCode::invalid_option, std::move(text), {}};
   };
+  const std::string lower = lower_case(name);
   for (const std::string_view prefix : {"sqlite_", "gpkg", "rtree_"})
-    if (lower_case(name).starts_with(prefix))
+    if (lower.starts_with(prefix))
       return refuse(
           fmt::format("no layer can be called '{}': a GeoPackage keeps names that begin "
                       "with '{}' for itself",

@@ -76,9 +76,9 @@ std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) co
 bool Contacts::touches_inside(std::uint32_t i, const Disk& disk) const {
   if (touches_all(i, disk)) return true;
   const double s = site::foot_parameter(site(i), disk.center);
-  // A disk outside of an arc's circle touches no more of it than an end.
-  const bool faces_arc = !site(i).is_arc() || site::carrier_distance(site(i), disk.center) > 0;
-  if (s > 0 && s < site(i).length) return faces_arc;
+  // A disk whose centre is behind an arc touches no more of it than an end.
+  if (s > 0 && s < site(i).length)
+    return !site(i).is_arc() || site::carrier_distance(site(i), disk.center) > 0;
   // At a smooth joint both touch, but for an arc whose own circle is smaller: see owner().
   const std::uint32_t end = s > 0 ? i : i - 1;
   return boundary_.has_arcs && element(end) == element(end + 1) && boundary_.is_smooth(end) &&

@@ -61,7 +61,8 @@ bool Decider::decide(Step& step, const Disk& from) {
 /// seems to pass first.
 bool Decider::both_pass(const Span& span, const Event& event) const {
   const std::uint32_t touched = event.touched(span);
-  return boundary_.has_arcs && (touched == span.right + 1 || touched + 1 == span.left) &&
+  return boundary_.has_arcs && event.kind != Event::Kind::none &&
+         (touched == span.right + 1 || touched + 1 == span.left) &&
          contacts_.passes_at(span, event.disk, span.right + 1) &&
          contacts_.passes_at(span, event.disk, span.left - 1);
 }
@@ -81,7 +82,7 @@ bool Decider::decide_exactly(Step& step, const Disk& from) {
   // What 256 bits leave open is measured in the end.
   if (!found || !(found->error <= context_.tolerance)) {
     if (both_pass(span, event)) return false;
-    lose(span, event.site);
+    lose(span, found ? found->site : event.touched(span));
   }
   if (!found) {
     if (is_exact) event = EventSearch(contacts_, span, from).next();

@@ -14,14 +14,15 @@ using Hit = Contacts::Hit;
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-/// Of growing or shrinking a disk by closed forms before that is left open; some three are usual.
+/// How often a disk is grown or shrunk by closed forms before its event is left open; about three
+/// rounds are usual.
 constexpr int most_rounds = 200;
 /// From this round on, one that shortens the way by less than half is followed by a part of the
 /// way.
 constexpr int slow_round = 2;
 /// How far beyond() may look, against the radius: there the bisector is still straight.
 constexpr double widest_window = 1e-7;
-/// In tolerances: the radius of a disk that is as good as a point of a planar graph.
+/// In tolerances: the radius of a disk that is as good as a point.
 constexpr double as_good_as_point = 8;
 
 }  // namespace

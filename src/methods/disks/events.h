@@ -137,8 +137,9 @@ class EventSearch {
   /// A disk on the way from an empty one to an event. Between two rows of vertices that approach
   /// each other, what intrudes most on a disk far ahead lets it come but one vertex earlier.
   Event part_of_way(double empty, const Event& event) const;
-  /// Where edges of a planar graph meet, a disk of no radius touches them all, and those between
-  /// the two sites reach into the disks before.
+  /// Whether an event's disk is as good as a point, with sites between the two. Where edges of a
+  /// planar graph meet, it touches them all, and those between reach into the disks before: closed
+  /// forms cannot tell which comes first.
   bool is_in_point(const Event& event) const;
   /// The disk a little further, where the touched site intrudes by half of the tolerance. A flat
   /// contact leaves its position open: many neighbours on a circle are touched by one disk within

@@ -103,7 +103,7 @@ class Exchange {
       // No disk does better than the level.
       const Real change = size_of(Real(level_ - before));
       if ((level_ > high && change <= level_ / 64) || has_strayed()) return Verdict::no;
-      if (level_ > low && level_ <= high && change <= Real(bound.noise)) return Verdict::open;
+      if (level_ > low && level_ <= high && change <= Real(bound.noise)) break;
       before = level_;
     }
     measure(contacts);
