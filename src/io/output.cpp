@@ -335,7 +335,7 @@ void OutputStream::put(std::string_view text) {
       return;
     }
   }
-  std::memcpy(buffer_.get() + used_, text.data(), text.size());
+  std::copy(text.begin(), text.end(), buffer_.get() + used_);
   used_ += text.size();
 }
 
