@@ -84,8 +84,8 @@ class Arc {
   bool is_beside(Vec2 p) const { return is_beside(p, from_center(p)); }
   /// Of the whole circle, positive on its left: see distance_to_carrier().
   double carrier_distance(Vec2 p) const { return carrier_distance(p, from_center(p)); }
-  /// The distance from the arc, negative where p lies on the circle's right; nearest to an end,
-  /// where it lies on the right of the tangent there: a disk ahead may be larger than the circle.
+  /// The distance from the arc, negative on the right of its circle, or, if an end is nearest to p,
+  /// on the right of the tangent there: a disk that touches an end may be larger than the circle.
   double signed_distance(Vec2 p) const;
   /// The same of two places.
   Pair signed_distances(const Pair& x, const Pair& y) const;

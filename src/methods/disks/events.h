@@ -47,8 +47,8 @@ class EventSearch {
 
   /// The first event that the two sites and their neighbours alone tell.
   Event by_neighbors();
-  /// What that comes to; never `far`. `none` where closed forms leave it open, with the last
-  /// contact that they had.
+  /// The event that follows from it; never `far`. `none` if closed forms do not decide, with the
+  /// last disk that they had, if any.
   Event next(const Event& by_neighbors);
   Event next() { return next(by_neighbors()); }
   /// What next() makes of such an event if asked_disk() is empty, and if that is all it asks for.

@@ -24,8 +24,8 @@ struct ExactEvent {
 /// The site in a span that a disk touches together with the span's two, and its disk, which keeps
 /// clear of all sites in the span. `from`: about the disk of the span's node; `hint`: a site to
 /// begin with, if it lies in the span; `is_exact`: whether the node is the one of its three sites.
-/// Where all disks of that kind reach over something, the first one, with an infinite error; none
-/// where the span has none.
+/// If all disks that touch three such sites reach over something, the first one along the bisector,
+/// with an infinite error; none if no disk touches a third site.
 std::optional<ExactEvent> next_exactly(const WalkContext& context, const Span& span,
                                        const Disk& from, std::uint32_t hint, bool is_exact);
 
